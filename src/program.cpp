@@ -100,6 +100,7 @@ void AddCommands(CLI::App* app) {
   AddCompletionCommand(app);
   AddManualCommand(app);
   NameNumbers(app);
+  RefuseOptionsAsValues(app);
   // After the commands, which would inherit it.
   app->footer(
       "Examples:\n"

@@ -9,6 +9,7 @@
 #include "base/choice_error.h"
 #include "base/ends_with.h"
 #include "base/error.h"
+#include "base/nearest_name.h"
 #include "envs/aircraft/aircraft_document.h"
 #include "envs/aircraft/derivative_aircraft_file.h"
 
@@ -79,7 +80,8 @@ SharedAircraft Find(const std::string& aircraft) {
   }
   std::string names;
   for (const std::string& name : AircraftNames()) names += (names.empty() ? "" : ", ") + name;
-  throw ChoiceError("unknown aircraft \"" + aircraft + "\"; known: " + names +
+  throw ChoiceError("unknown aircraft \"" + aircraft + "\"" +
+                    DidYouMean(aircraft, AircraftNames()) + "; known: " + names +
                     ", or the path of a file, FILE.json");
 }
 

@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <optional>
-#include <system_error>
 
 #include "base/ends_with.h"
 #include "base/fnv_hash.h"
@@ -50,17 +48,11 @@ struct PolicyArgument {
   bool is_of_other_aircraft = false;
 };
 
-/// Whether a policy is there at `path`, or untrained ones are meant.
-bool IsThere(const std::string& path) {
-  std::error_code failure;
-  return path == kUntrained || std::filesystem::exists(PolicyFileOf(path), failure);
-}
-
 /// Throws UsageError if `file` is not there, but would be without what follows its last '@'.
 void RequireKnownSuffix(const std::string& file, const std::string& name) {
   const std::size_t at = file.rfind('@');
   if (at == std::string::npos || at == 0 || file.find('/', at) != std::string::npos) return;
-  if (IsThere(file) || !IsThere(file.substr(0, at))) return;
+  if (IsPolicyThere(file) || !IsPolicyThere(file.substr(0, at))) return;
   const std::string suffix = file.substr(at);
   const std::vector<std::string> known = {kSampledSuffix, kOtherAircraftSuffix};
   throw UsageError(fmt::format("agent {}: unknown suffix {}{}; known: {}", name, suffix,
@@ -71,7 +63,7 @@ void RequireKnownSuffix(const std::string& file, const std::string& name) {
 PolicyArgument WithoutSuffixes(const std::string& name) {
   PolicyArgument argument{ArgumentOf(name)};
   const auto takes = [&argument](const std::string& suffix) {
-    if (IsThere(argument.file) || !EndsWith(argument.file, suffix)) return false;
+    if (IsPolicyThere(argument.file) || !EndsWith(argument.file, suffix)) return false;
     argument.file.resize(argument.file.size() - suffix.size());
     return true;
   };
@@ -90,7 +82,7 @@ PolicyArgument PolicyArgumentOf(const std::string& name) {
 
 /// Whether `name` is that of a policy that is not there.
 bool IsMissingPolicy(const std::string& name) {
-  return KindOf(name) == kPolicy && !IsThere(WithoutSuffixes(name).file);
+  return KindOf(name) == kPolicy && !IsPolicyThere(WithoutSuffixes(name).file);
 }
 
 /// Where the name that begins at `begin` ends: at the next comma, but for the path of a policy that
@@ -150,7 +142,7 @@ std::string Listed(const std::vector<AgentForm>& forms) {
 
 bool IsOtherAgent(const std::string& policy) {
   const std::string kind = KindOf(policy);
-  return (kind == kAutopilot || kind == kRandom || kind == kZero) && !IsThere(policy);
+  return (kind == kAutopilot || kind == kRandom || kind == kZero) && !IsPolicyThere(policy);
 }
 
 bool IsAutopilot(const std::string& name) { return KindOf(name) == kAutopilot; }
@@ -243,8 +235,11 @@ Agent FindAgent(const std::string& name, const ProgramConfig& config, std::uint6
   if (name == kZero) return Agent::Zero();
   if (IsAutopilot(name)) return AutopilotAgent(name, config.train.env);
   if (name == "idle") throw UsageError("agent idle is now called zero");
-  if (name == kUntrained || EndsWith(name, ".skein") || IsRunDirectory(name)) {
-    throw UsageError(fmt::format("unknown agent {}; did you mean {}:{}?", name, kPolicy, name));
+  const bool is_path = name.find_first_of(":=") == std::string::npos;
+  const bool is_policy = name == kUntrained || EndsWith(name, ".skein") || IsRunDirectory(name);
+  const std::string policy = is_policy ? name : PolicyMeant(name);
+  if (is_path && !policy.empty()) {
+    throw UsageError(fmt::format("unknown agent {}; did you mean {}:{}?", name, kPolicy, policy));
   }
   throw UsageError(fmt::format("unknown agent {}{}; known agents: {}", name,
                                DidYouMean(kind, {kAutopilot, kPolicy, kRandom, kZero}),

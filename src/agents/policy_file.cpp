@@ -3,20 +3,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstring>
 #include <filesystem>
+#include <system_error>
+#include <vector>
 
+#include "base/ends_with.h"
 #include "base/error.h"
+#include "base/nearest_name.h"
 #include "envs/vec_env.h"
 #include "src/config/configuration.h"
 #include "src/config/usage_error.h"
 #include "src/files/installed_file.h"
+#include "src/files/plain_line.h"
+#include "src/files/shell_text.h"
 #include "src/run/require_run.h"
 #include "src/run/run_directory.h"
 #include "train/policy/policy_parameters.h"
 
 namespace skein {
-
 namespace {
+
+constexpr const char* kPolicyEnding = ".skein";
 
 /// `path`; of policies/NAME that the working directory lacks, the policy that came with the
 /// program.
@@ -26,30 +35,59 @@ std::string PathOrInstalledPolicy(const std::string& path) {
   return installed.empty() ? path : installed;
 }
 
-/// The policy that is there and was meant by `path`, which is not: with the ending of policies, of
-/// the shipped ones, or both. Empty if there is none.
-std::string PolicyMeant(const std::string& path) {
-  for (const std::string& meant :
-       {path + ".skein", kPoliciesRoot + path, kPoliciesRoot + path + ".skein"}) {
-    if (std::filesystem::is_regular_file(PathOrInstalledPolicy(meant))) return meant;
-  }
-  return "";
+bool IsFile(const std::string& path) {
+  std::error_code failure;
+  return std::filesystem::is_regular_file(PathOrInstalledPolicy(path), failure);
 }
 
-/// `path`, or the installed policy of its name; throws UsageError if neither is there and another
-/// was meant. Whoever reads it complains of others that are not there.
-std::string ExistingPolicy(const std::string& path) {
-  const std::string file = PathOrInstalledPolicy(path);
-  if (path == kUntrained || std::filesystem::exists(file)) return file;
-  const std::string meant = PolicyMeant(path);
-  if (meant.empty()) return file;
-  throw UsageError(fmt::format("{}: no such file or run; did you mean {}?", path, meant));
+/// The names of the policies in `directory`, without their ending.
+std::vector<std::string> PoliciesIn(const std::string& directory) {
+  std::vector<std::string> names;
+  std::error_code failure;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, failure)) {
+    if (entry.path().extension() == kPolicyEnding) names.push_back(entry.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace
 
+bool IsPolicyThere(const std::string& path) {
+  std::error_code failure;
+  return path == kUntrained || std::filesystem::exists(PathOrInstalledPolicy(path), failure);
+}
+
+std::string PolicyMeant(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  const bool is_name = slash == std::string::npos;
+  std::string run = fmt::format("{}/{}", kRunsRoot, path);
+  if (is_name && IsRunDirectory(run)) return run;
+  std::string name = is_name ? path : path.substr(slash + 1);
+  if (EndsWith(name, kPolicyEnding)) name.resize(name.size() - std::strlen(kPolicyEnding));
+  const std::vector<std::string> directories =
+      is_name ? std::vector<std::string>{"./", kPoliciesRoot}
+              : std::vector<std::string>{path.substr(0, slash + 1)};
+  for (const std::string& directory : directories) {
+    std::string meant = directory + name + kPolicyEnding;
+    if (IsFile(meant)) return meant;
+  }
+  for (const std::string& directory : directories) {
+    const std::string nearest = NearestName(name, PoliciesIn(directory));
+    if (!nearest.empty()) return directory + nearest + kPolicyEnding;
+  }
+  return "";
+}
+
 std::string PolicyFileOf(const std::string& path) {
-  if (!std::filesystem::is_directory(path)) return ExistingPolicy(path);
+  if (!IsPolicyThere(path)) {
+    const std::string meant = PolicyMeant(path);
+    if (!meant.empty()) {
+      throw UsageError(fmt::format("{}: no such file or run; did you mean {}?", PlainLine(path),
+                                   ShellWord(PlainLine(meant))));
+    }
+  }
+  if (!std::filesystem::is_directory(path)) return PathOrInstalledPolicy(path);
   RequireRun(path);
   const std::string checkpoints = path + "/checkpoints";
   for (const char* name : {"/policy-best.skein", "/policy-final.skein"}) {

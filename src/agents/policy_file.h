@@ -17,11 +17,19 @@ inline constexpr const char* kUntrained = "untrained";
 /// Where the shipped policies lie: in the working directory, or else in the installation.
 inline constexpr const char* kPoliciesRoot = "policies/";
 
+/// Whether a file or directory is there for `path`, or it is kUntrained.
+bool IsPolicyThere(const std::string& path);
+
+/// The policy or run that was meant by `path`, where nothing is: policies/heading.skein by
+/// "heading", by "policies/heading" and by "policies/heding.skein", and runs/first by "first".
+/// Empty if none is near.
+std::string PolicyMeant(const std::string& path);
+
 /// The file of the policy that `path` stands for: of the directory of a run its best policy, else
 /// the final one, else the newest checkpoint; of policies/NAME that is not there, the policy of
 /// that name that was installed with the program; otherwise `path` itself. Throws Error on a
-/// directory that holds no run, or a run that has not saved a policy yet, and UsageError on the
-/// name of a policy, "heading", in place of its file.
+/// directory that holds no run, or a run that has not saved a policy yet, and UsageError if
+/// nothing is there and PolicyMeant knows what was meant.
 std::string PolicyFileOf(const std::string& path);
 
 /// The files that are read of the policy that `path` stands for: those of the run, or the file of

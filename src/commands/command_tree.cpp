@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/nearest_name.h"
+#include "src/commands/words_of_others.h"
 
 namespace skein {
 
@@ -20,6 +21,26 @@ std::vector<std::string> OptionNames(const CLI::App& app) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   return names;
+}
+
+bool HasOption(const CLI::App& app, const std::string& option) {
+  return app.get_option_no_throw(option) != nullptr;
+}
+
+void RefuseOptionsAsValues(CLI::App* app) {
+  for (CLI::Option* option : app->get_options()) {
+    // Before its other checks.
+    option->transform(CLI::Validator(
+        [app](const std::string& value) {
+          const bool is_option =
+              value.rfind("--", 0) == 0 || (value.size() == 2 && HasOption(*app, value));
+          return is_option ? fmt::format("a value is missing before {}", value) : std::string();
+        },
+        ""));
+  }
+  for (CLI::App* command : app->get_subcommands([](const CLI::App*) { return true; })) {
+    RefuseOptionsAsValues(command);
+  }
 }
 
 void NameNumbers(CLI::App* app) {
@@ -43,7 +64,9 @@ const CLI::App* FindCommand(const CLI::App& app, const std::string& name) {
 std::string UnknownCommand(const CLI::App& app, const std::string& name) {
   std::vector<std::string> names;
   for (const CLI::App* command : CommandsOf(app)) names.push_back(command->get_name());
-  return fmt::format("unknown command {}{}; known commands: {}", name, DidYouMean(name, names),
+  std::string meant = app.get_parent() == nullptr ? CommandMeantElsewhere(name) : "";
+  if (meant.empty()) meant = DidYouMean(name, names);
+  return fmt::format("unknown command {}{}; known commands: {}", name, meant,
                      fmt::join(names, ", "));
 }
 

@@ -13,6 +13,13 @@ std::vector<const CLI::App*> CommandsOf(const CLI::App& app);
 /// The options of a command by their long names, "--threads"; positional arguments are left out.
 std::vector<std::string> OptionNames(const CLI::App& app);
 
+/// Whether the command has `option`, "--threads" or "-o".
+bool HasOption(const CLI::App& app, const std::string& option);
+
+/// Makes `app` and the commands below it refuse an option in place of another one's value, which
+/// the library would take: --out --threads 2.
+void RefuseOptionsAsValues(CLI::App* app);
+
 /// Calls values of `app` and the commands below it NUMBER that the library calls FLOAT, INT or
 /// UINT.
 void NameNumbers(CLI::App* app);

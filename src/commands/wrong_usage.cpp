@@ -6,19 +6,22 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
-#include <initializer_list>
 #include <sstream>
-#include <system_error>
+#include <utility>
 
 #include "base/ends_with.h"
 #include "base/field_list.h"
 #include "base/nearest_name.h"
 #include "src/commands/command_tree.h"
+#include "src/commands/words_of_others.h"
+#include "src/config/conditions.h"
 #include "src/config/other_names.h"
+#include "src/config/presets.h"
 #include "src/config/program_config.h"
 #include "src/config/settings.h"
 #include "src/files/plain_line.h"
+#include "src/files/shell_text.h"
+#include "src/run/run_directory.h"
 
 namespace skein {
 namespace {
@@ -110,11 +113,6 @@ std::string WrongOptions(const CLI::App& command, const CLI::ParseError& error) 
   return text;  // a ValidationError, whose words are the program's own
 }
 
-bool Takes(const CLI::App& command, const char* option) {
-  const std::vector<std::string> options = OptionNames(command);
-  return std::count(options.begin(), options.end(), option) > 0;
-}
-
 /// The task that was given, as an argument or by --task; empty if none was.
 std::string TaskOf(const CLI::App& command) {
   for (const char* name : {"task", "--task"}) {
@@ -134,132 +132,135 @@ bool Heeds(const CLI::App& command, const Field& field) {
   return field.key.rfind("env.", 0) == 0 && !field.is_training_only;
 }
 
-/// How the command is told the setting: by an option of its own, or by --set.
-std::string OptionOf(const CLI::App& command, const std::string& key) {
-  if (key == "run.total_steps" && Takes(command, "--steps")) return "--steps";
+/// How the command is told the setting: by an option of its own, or by --set; without a `value` it
+/// is VALUE.
+std::string OptionOf(const CLI::App& command, const std::string& key, const std::string& value) {
+  if (key == "run.total_steps" && HasOption(command, "--steps")) return "--steps";
   std::string option = "--" + key.substr(key.rfind('.') + 1);
   std::replace(option.begin(), option.end(), '_', '-');
-  return Takes(command, option.c_str()) ? option : "--set " + key + "=VALUE";
+  if (HasOption(command, option)) return option;
+  return fmt::format("--set {}={}", key, value.empty() ? "VALUE" : ShellWord(PlainLine(value)));
 }
 
-/// "; did you mean --set ppo.gamma=VALUE?" for an option that is called as a key is, here or in
-/// other PPO implementations; empty if none is.
-std::string KeyMeant(const CLI::App& command, const std::string& option) {
-  if (!Takes(command, "--set")) return "";
+/// "; did you mean --set ppo.gamma=0.9?" for an option that is called as a key is, here or in other
+/// PPO implementations; empty if none is.
+std::string KeyMeant(const CLI::App& command, const std::string& option, const std::string& value) {
+  if (!HasOption(command, "--set")) return "";
   ProgramConfig config;
   std::vector<Field> fields = FieldsOf(config);
   fields.erase(std::remove_if(fields.begin(), fields.end(),
                               [&command](const Field& field) { return !Heeds(command, field); }),
                fields.end());
   MeantSetting meant = FindMeantSetting(fields, option);
-  if (!meant.name.empty()) meant.name = OptionOf(command, meant.name);
+  if (meant.name.empty()) return "";
+  // A value that means something else elsewhere is not repeated.
+  meant.name = OptionOf(command, meant.name, meant.difference.empty() ? value : "");
   return DidYouMean(meant);
+}
+
+/// "; did you mean --condition windy=hard?" for --windy and windy; empty if that is no condition.
+std::string ConditionMeant(const CLI::App& command, const std::string& option,
+                           const std::string& value) {
+  if (!HasOption(command, "--condition")) return "";
+  for (const ConditionForm& condition : ConditionForms()) {
+    if (WrittenAsKey(option) != condition.name) continue;
+    return fmt::format("; did you mean --condition {}={}?", condition.name,
+                       value.empty() ? "LEVEL" : ShellWord(PlainLine(value)));
+  }
+  return "";
 }
 
 /// "; did you mean --action-repeat?" for --action_repeat, and --altitude-ft for --altitude; empty
 /// if the command has no such option.
 std::string OtherwiseWritten(const CLI::App& command, const std::string& option) {
-  const std::string written = WrittenAsKey(option);
   for (const std::string& own : OptionNames(command)) {
-    const std::string own_written = WrittenAsKey(own);
-    if (own_written == written || own_written.rfind(written + "_", 0) == 0) {
-      return "; did you mean " + own + "?";
+    if (WrittenAsKey(own) == WrittenAsKey(option) || IsInUnitOf(own, option)) {
+      return DidYouMeanOption(option, own);
     }
   }
   return "";
+}
+
+/// The option whose name is near, the dashes apart.
+std::string NearestOption(const CLI::App& command, const std::string& option) {
+  const std::size_t begin = option.find_first_not_of('-');
+  if (begin == std::string::npos) return "";
+  std::vector<std::string> names;
+  for (const std::string& own : OptionNames(command)) names.push_back(own.substr(2));
+  const std::string nearest = NearestName(option.substr(begin), names);
+  return nearest.empty() ? "" : DidYouMeanOption(option, "--" + nearest);
 }
 
 /// Whether the command takes `option`, "--task", as an argument without a name.
 bool TakesWithoutName(const CLI::App& command, const std::string& option) {
-  const std::vector<const CLI::Option*> options = command.get_options();
-  return std::any_of(options.begin(), options.end(), [&option](const CLI::Option* argument) {
-    return argument->get_positional() && "--" + argument->get_name(true) == option;
-  });
+  const std::size_t begin = std::min(option.find_first_not_of('-'), option.size());
+  const CLI::Option* const argument = command.get_option_no_throw(option.substr(begin));
+  return argument != nullptr && argument->get_positional();
 }
 
-bool IsOneOf(const std::string& name, std::initializer_list<const char*> names) {
-  return std::find(names.begin(), names.end(), WrittenAsKey(name)) != names.end();
-}
-
-/// What stands here for options of other training programs; empty if nothing is known of `name`.
-std::string OptionElsewhere(const CLI::App& command, const std::string& name) {
-  if (IsOneOf(name, {"device", "gpu", "gpus", "cuda"})) {
-    return "; Skein computes on the CPU, with --threads threads";
-  }
-  if (IsOneOf(name, {"env", "env_id", "env_name"}) && TakesWithoutName(command, "--task")) {
-    return "; the task is written alone, without " + name;
-  }
-  if (IsOneOf(name, {"exp_name", "experiment_name", "run_name", "name", "log_dir", "logdir",
-                     "output_dir", "save_dir", "save_path"}) &&
-      Takes(command, "--out")) {
-    return "; did you mean --out?";
-  }
-  const bool is_policy = IsOneOf(name, {"model", "model_path", "checkpoint", "checkpoint_path",
-                                        "ckpt", "load", "load_run", "load_path", "weights"});
-  if (is_policy && Takes(command, "--policy")) return "; did you mean --policy?";
-  if (is_policy && Takes(command, "--resume")) {
-    return "; --resume goes on with a run, and --from starts from a policy";
-  }
-  if (IsOneOf(name, {"wandb", "wandb_project", "wandb_project_name", "track", "tensorboard",
-                     "tensorboard_log"}) &&
-      command.get_name() == "train") {
-    return "; every run writes TensorBoard's events and metrics.csv";
-  }
-  return "";
-}
-
-/// What was meant by an option that the command does not have: of two commands that fly policies,
-/// one is told of a policy and the other of agents. Empty if nothing is near.
-std::string OptionMeant(const CLI::App& command, const std::string& name) {
-  if (name == "--controller") return "; it is now called --low-level";
-  if (name == "--policy" && Takes(command, "--agents")) {
-    return "; did you mean --agents policy:FILE_OR_RUN?";
-  }
-  if (name == "--agents" && Takes(command, "--policy")) {
-    return "; it flies one --policy, and skein compare several agents";
-  }
-  if (TakesWithoutName(command, name)) return "; its value is written alone, without " + name;
-  for (const auto& find : {OptionElsewhere, OtherwiseWritten, KeyMeant}) {
-    std::string meant = find(command, name);
+/// What was meant by an option that the command does not have, and by its value if that is known.
+/// Empty if nothing is near.
+std::string OptionMeant(const CLI::App& command, const std::string& name,
+                        const std::string& value) {
+  for (const std::string& meant :
+       {OptionMeantElsewhere(command, name), OtherwiseWritten(command, name),
+        ConditionMeant(command, name, value), KeyMeant(command, name, value)}) {
     if (!meant.empty()) return meant;
   }
-  return DidYouMean(name, OptionNames(command));
+  return NearestOption(command, name);
+}
+
+/// `text` in what stands before the first '=', and what behind it.
+std::pair<std::string, std::string> SplitAssignment(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return {text, ""};
+  return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
 std::string UnknownOption(const CLI::App& command, const std::string& argument) {
-  const std::string name = argument.substr(0, argument.find('='));
-  return fmt::format("unknown option {}{}", PlainLine(argument), OptionMeant(command, name));
+  const auto [name, value] = SplitAssignment(argument);
+  const std::string meant = TakesWithoutName(command, name)
+                                ? "; its value is written alone, without " + name
+                                : OptionMeant(command, name, value);
+  return fmt::format("unknown option {}{}", PlainLine(argument), meant);
 }
 
-/// What was meant by an argument of a command that takes no more: a policy with the option that
-/// takes it, the value of --set KEY VALUE, or KEY=VALUE without --set. Empty if nothing is near.
+/// "; did you mean --policy a.skein?" for the policy or run `argument`; empty if the command takes
+/// none.
+std::string PolicyOption(const CLI::App& command, const std::string& argument) {
+  const std::string word = ShellWord(PlainLine(argument));
+  if (HasOption(command, "--policy")) return fmt::format("; did you mean --policy {}?", word);
+  if (HasOption(command, "--agents")) {
+    return fmt::format("; did you mean --agents policy:{}?", word);
+  }
+  return HasOption(command, "--from") ? fmt::format("; did you mean --from {}?", word) : "";
+}
+
+/// What was meant by an argument of a command that takes no more: a policy or a task with the
+/// option that takes it, KEY=VALUE without --set, or the value of --set KEY VALUE. Empty if nothing
+/// is near.
 std::string ArgumentMeant(const CLI::App& command, const std::string& argument) {
-  std::error_code failure;
-  if (EndsWith(argument, ".skein") || std::filesystem::is_directory(argument, failure)) {
-    const char* const option = Takes(command, "--policy")   ? "--policy "
-                               : Takes(command, "--agents") ? "--agents policy:"
-                                                            : "";
-    return *option == '\0' ? "" : fmt::format("; did you mean {}{}?", option, argument);
+  if (EndsWith(argument, ".skein") || IsRunDirectory(argument)) {
+    return PolicyOption(command, argument);
   }
-  if (!Takes(command, "--set")) return "";
-  if (const std::size_t equals = argument.find('='); equals != std::string::npos) {
-    return OptionMeant(command, "--" + argument.substr(0, equals));
+  const std::vector<std::string> tasks = PresetTasks();
+  if (HasOption(command, "--task") && std::count(tasks.begin(), tasks.end(), argument) > 0) {
+    return fmt::format("; did you mean --task {}?", argument);
   }
-  for (const std::string& assignment : command.get_option("--set")->results()) {
-    if (assignment.find('=') != std::string::npos) continue;
-    return fmt::format("; did you mean --set {}={}?", assignment, argument);
+  if (const auto [name, value] = SplitAssignment(argument); !value.empty()) {
+    return OptionMeant(command, "--" + name, value);
+  }
+  for (const auto& [option, meant] :
+       {std::pair("--set", &KeyMeant), std::pair("--condition", &ConditionMeant)}) {
+    if (!HasOption(command, option)) continue;
+    for (const std::string& assignment : command.get_option(option)->results()) {
+      if (assignment.find('=') == std::string::npos) return meant(command, assignment, "");
+    }
   }
   return "";
 }
 
-/// An argument of a command that takes no more; it is the value of an option that an option before
-/// it took for its own: --preset --threads 1.
 std::string Unexpected(const CLI::App& command, const std::string& argument) {
-  for (const CLI::Option* option : GivenOptions(command)) {
-    for (const std::string& value : option->results()) {
-      if (Takes(command, value.c_str())) return NameOf(*option) + " needs a value";
-    }
-  }
   return fmt::format("unexpected argument {}{}", PlainLine(argument),
                      ArgumentMeant(command, argument));
 }
@@ -276,7 +277,9 @@ std::string WhatIsWrong(const CLI::App& command, const CLI::ParseError& error) {
     if (argument.rfind('-', 0) != 0) continue;
     return UnknownOption(command, argument);
   }
-  return unknown.empty() ? WrongOptions(command, error) : Unexpected(command, unknown.front());
+  // A value that is no value explains what is left over: --out --threads 2.
+  const bool is_of_options = unknown.empty() || error.get_name() == "ValidationError";
+  return is_of_options ? WrongOptions(command, error) : Unexpected(command, unknown.front());
 }
 
 }  // namespace
@@ -287,8 +290,8 @@ std::string WrongUsage(const CLI::App& program, const CLI::ParseError& error) {
   for (const std::string& argument : program.remaining()) {
     if (&deepest == &program || argument.rfind('-', 0) != 0) continue;
     const std::string name = argument.substr(0, argument.find('='));
-    const std::string wrong = Takes(deepest, name.c_str()) ? name + " is written behind the command"
-                                                           : UnknownOption(deepest, argument);
+    const std::string wrong = HasOption(deepest, name) ? name + " is written behind the command"
+                                                       : UnknownOption(deepest, argument);
     return fmt::format("{} (see {} --help)", wrong, CommandPath(program));
   }
   return fmt::format("{} (see {} --help)", WhatIsWrong(deepest, error), CommandPath(program));

@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 
 namespace skein {
 namespace {
@@ -17,8 +18,8 @@ constexpr const char* kDigits = "0123456789.";
 }  // namespace
 
 void LevelRequest::Refuse(const std::string& part) const {
-  throw Error(fmt::format("--condition {}={}: cannot read \"{}\"; {} takes {}", name, level, part,
-                          name, form));
+  throw Error(fmt::format("--condition {}={}: cannot read \"{}\"{}; {} takes {}", name, level, part,
+                          DidYouMean(part, {"mild", "middle", "hard"}), name, form));
 }
 
 void LevelRequest::RefuseUnit(const std::string& number, const std::string& unit,
@@ -27,7 +28,8 @@ void LevelRequest::RefuseUnit(const std::string& number, const std::string& unit
   for (const Unit& one : units) {
     if (one.suffix[0] != '\0') known.emplace_back(one.suffix);
   }
-  if (known.empty()) Refuse(number);
+  const bool is_unit = unit.find_first_not_of("abcdefghijklmnopqrstuvwxyz/%") == std::string::npos;
+  if (known.empty() || !is_unit) Refuse(number);
   throw Error(fmt::format("--condition {}={}: {} has the unknown unit {}; known: {}", name, level,
                           number, unit, fmt::join(known, ", ")));
 }

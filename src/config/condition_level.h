@@ -24,7 +24,7 @@ struct LevelRequest {
 
   /// Throws Error: `part` of the level cannot be read.
   [[noreturn]] void Refuse(const std::string& part) const;
-  /// Throws Error: `number`, "10mps", has a unit that is none of these.
+  /// Throws Error: `number`, "10mps", has a unit that is none of these, or ends in what is no unit.
   [[noreturn]] void RefuseUnit(const std::string& number, const std::string& unit,
                                const Units& units) const;
   /// Throws Error: a number needs one of the units.

@@ -10,6 +10,7 @@ TEST(NearestName, FindsWhatWasMisspelt) {
   EXPECT_EQ(NearestName("hedding", {"control", "heading", "tracking"}), "heading");
   EXPECT_EQ(NearestName("zreo", {"random", "zero"}), "zero");
   EXPECT_EQ(NearestName("trian", {"train", "trim"}), "train");
+  EXPECT_EQ(NearestName("HEADING", {"control", "heading"}), "heading");
   EXPECT_EQ(NearestName("gamma", {"ppo.gae_lambda", "ppo.gamma"}), "ppo.gamma");
 }
 

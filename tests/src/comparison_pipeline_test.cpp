@@ -365,6 +365,7 @@ TEST_F(ComparisonPipeline, WrongAgentsAreErrorsOfOneLine) {
       {"idle", "agent idle is now called zero"},
       {"policies/a.skein", "unknown agent policies/a.skein; did you mean policy:policies/a.skein?"},
       {"untrained", "unknown agent untrained; did you mean policy:untrained?"},
+      {"polcy:a.skein", "unknown agent polcy:a.skein; did you mean policy?; known agents: "},
       {"autopilot:agressive", "unknown autopilot \"agressive\"; did you mean aggressive?; known: "},
       {"autopilot:lazy", "unknown autopilot \"lazy\"; known: public, traditional, aggressive"},
       {"policy", "policy: needs a file or a run"},
@@ -427,7 +428,9 @@ TEST_F(ComparisonPipeline, PathsOfPoliciesMayHaveCommasAndEndAsSuffixes) {
   const std::string commas = "policy:" + (scratch_ / "a, b,c.skein");
   const std::string sampled = "policy:" + (scratch_ / "run@sampled");
   const std::string drawn = sampled + "@sampled";
-  for (const std::string& policy : {commas, sampled}) {
+  // What stands before the first comma is near another policy.
+  const std::string near = "policy:" + (scratch_ / "a.skein");
+  for (const std::string& policy : {commas, sampled, near}) {
     std::filesystem::copy_file(SKEIN_SOURCE "/policies/heading.skein", policy.substr(7));
   }
   const nlohmann::json agents = Compare("zero," + commas + "," + sampled + "," + drawn)["agents"];

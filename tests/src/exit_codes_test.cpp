@@ -368,10 +368,17 @@ TEST(ExitCodes, WhatIsTypedWronglyIsSaidInTheProgramsOwnWords) {
        "--help-keys=foo: give --help-keys or --help-keys=markdown"},
       {{"eval", "policies/heading.skein"},
        "unexpected argument policies/heading.skein; did you mean --policy policies/heading.skein?"},
-      {{"eval", "heading"}, "unexpected argument heading (see skein eval --help)"},
+      {{"eval", "heading"}, "unexpected argument heading; did you mean --task heading?"},
       {{"eval", "--policy", SKEIN_SOURCE "/policies/heading"},
        SKEIN_SOURCE "/policies/heading: no such file or run; did you mean " SKEIN_SOURCE
                     "/policies/heading.skein?"},
+      {{"eval", "--policy", SKEIN_SOURCE "/policies/heding.skein"},
+       SKEIN_SOURCE "/policies/heding.skein: no such file or run; did you mean " SKEIN_SOURCE
+                    "/policies/heading.skein?"},
+      {{"eval", "--policy", "x.skein", "--json", "--sampled"},
+       "--json: a value is missing before --sampled (see skein eval --help)"},
+      {{"fdm", "fly", "--commands", "-o", "x.csv"},
+       "--commands: a value is missing before -o (see skein fdm fly --help)"},
       {{"compare", "a.skein"},
        "unexpected argument a.skein; did you mean --agents policy:a.skein?"},
       {{"compare", "--policy", "a.skein"},
@@ -392,10 +399,11 @@ TEST(ExitCodes, WhatIsTypedWronglyIsSaidInTheProgramsOwnWords) {
       {{"fdm", "eval", "--in", "x", "--out", "y", "--precision", "float"},
        "--precision: unknown float; did you mean float32?; known: float32, float64"},
       {{"fdm", "trim", "--altitude-ft", "0", "--speed-fps", "500", "--aircraft", "f17"},
-       "unknown aircraft \"f17\"; known: aerosonde, cessna172, f16"},
+       "unknown aircraft \"f17\"; did you mean f16?; known: aerosonde, cessna172, f16"},
       {{"train", "heading", "--aircraft", "f17"},
-       "unknown aircraft \"f17\"; known: aerosonde, cessna172, f16"},
-      {{"aircraft", "tune", "f17"}, "unknown aircraft \"f17\"; known: aerosonde, cessna172, f16"}};
+       "unknown aircraft \"f17\"; did you mean f16?; known: aerosonde, cessna172, f16"},
+      {{"aircraft", "tune", "f17"},
+       "unknown aircraft \"f17\"; did you mean f16?; known: aerosonde, cessna172, f16"}};
   for (const auto& [arguments, message] : wrong) {
     const ProgramResult result = CallSkein(arguments);
     EXPECT_EQ(result.exit_code, 2) << message;

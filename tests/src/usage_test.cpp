@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line: help, wrong usage, and the commands without a pipeline of their own.
+// The command line: help, what is refused, and the commands without a pipeline of their own.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -380,28 +380,6 @@ TEST(Usage, JsonMayGoToTheStandardOutput) {
   EXPECT_THAT(result.output, HasSubstr("libtorch  "));
 }
 
-TEST(Usage, UnknownCommandsSuggestTheNearest) {
-  EXPECT_EQ(
-      CallSkein({"trian", "heading"}).error,
-      "skein: error: unknown command trian; did you mean train?; known commands: train, eval, "
-      "compare, replay, study, plot, report, fdm, aircraft, export, bench, list, info, help, "
-      "completion, man (see skein --help)\n");
-  EXPECT_THAT(CallSkein({"fdm", "float"}).error,
-              HasSubstr("unknown command float; known commands: trim, linearise, sweep, fly, eval, "
-                        "simulate (see skein fdm"));
-}
-
-TEST(Usage, OptionsOfAnUnknownCommandAreNotBlamed) {
-  EXPECT_THAT(CallSkein({"trian", "heading", "--steps", "1"}).error,
-              HasSubstr("unknown command trian; did you mean train?"));
-  EXPECT_THAT(CallSkein({"fdm", "trimm", "--altitude-ft", "1"}).error,
-              HasSubstr("unknown command trimm; did you mean trim?"));
-  EXPECT_THAT(CallSkein({"plot", "spaces", "--policy", "x"}).error,
-              HasSubstr("unknown command spaces; did you mean space?"));
-  EXPECT_THAT(CallSkein({"fdm", "--altitude-ft", "1"}).error,
-              HasSubstr("unknown option --altitude-ft"));
-}
-
 TEST(Usage, RatesOfTheSimulatorLineUp) {
   const ProgramResult result =
       CallSkein({"bench", "sim", "--num-aircraft", "64", "--steps", "2", "--threads", "1"});
@@ -415,97 +393,9 @@ TEST(Usage, RatesOfTheSimulatorLineUp) {
   EXPECT_EQ(columns.size(), 1u) << result.output;
 }
 
-TEST(Usage, UnknownOptionsSuggestTheNearest) {
-  EXPECT_EQ(
-      CallSkein({"train", "heading", "--stpes", "5"}).error,
-      "skein: error: unknown option --stpes; did you mean --steps? (see skein train --help)\n");
-  // Though the misspelt one is required.
-  EXPECT_THAT(CallSkein({"fdm", "trim", "--altitude", "5", "--speed-fps", "500"}).error,
-              HasSubstr("unknown option --altitude; did you mean --altitude-ft?"));
-}
-
-std::string Complaint(const std::vector<std::string>& arguments) {
-  return CallSkein(arguments).error;
-}
-
-TEST(Usage, UnknownOptionsThatAreKeysNameTheSetting) {
-  EXPECT_THAT(Complaint({"train", "heading", "--learning-rate", "5"}),
-              HasSubstr("did you mean --set ppo.learning_rate=VALUE?"));
-  EXPECT_THAT(Complaint({"train", "heading", "--ppo.gamma=0.9"}),
-              HasSubstr("did you mean --set ppo.gamma=VALUE?"));
-  EXPECT_THAT(Complaint({"train", "heading", "--num-envs", "5"}),
-              HasSubstr("did you mean --set ppo.num_aircraft=VALUE?"));
-  EXPECT_THAT(Complaint({"bench", "iteration", "--num_envs", "5"}),
-              HasSubstr("did you mean --set ppo.num_aircraft=VALUE?"));
-  for (const char* steps : {"--total-timesteps", "--total_steps"}) {
-    EXPECT_THAT(Complaint({"train", "heading", steps, "5"}), HasSubstr("did you mean --steps"));
-  }
-  EXPECT_THAT(Complaint({"train", "--task", "heading"}),
-              HasSubstr("unknown option --task; its value is written alone, without --task"));
-  EXPECT_THAT(Complaint({"train", "--env-id", "heading"}),
-              HasSubstr("the task is written alone, without --env-id"));
-  EXPECT_THAT(Complaint({"train", "heading", "--device", "cuda"}),
-              HasSubstr("unknown option --device; Skein computes on the CPU"));
-  EXPECT_THAT(Complaint({"--threads", "2", "train", "heading"}),
-              HasSubstr("--threads is written behind the command"));
-  EXPECT_THAT(Complaint({"--device", "cuda", "train", "heading"}),
-              HasSubstr("unknown option --device; Skein computes on the CPU"));
-}
-
-TEST(Usage, UnknownOptionsNameNoSettingThatWouldBeRefused) {
-  EXPECT_THAT(Complaint({"train", "control", "--dwell-s", "5"}),
-              HasSubstr("did you mean --set env.control.dwell_s=VALUE?"));
-  for (const char* training : {"--gamma", "--lr", "--training-noise-max", "--task-file-hash"}) {
-    EXPECT_THAT(Complaint({"eval", "--policy", "untrained", training, "5"}),
-                Not(HasSubstr("--set")))
-        << training;
-  }
-  EXPECT_THAT(Complaint({"eval", "--policy", "untrained", "--max-episode-steps", "5"}),
-              HasSubstr("did you mean --set env.time_limit_steps=VALUE (control steps; "));
-  for (const char* repeat : {"--action_repeat", "--frame-skip"}) {
-    EXPECT_THAT(Complaint({"bench", "sim", repeat, "5"}),
-                HasSubstr("did you mean --action-repeat?"));
-  }
-}
-
-TEST(Usage, OptionsOfOtherTrainersNameWhatStandsForThem) {
-  const auto train = [](const char* option) { return Complaint({"train", "heading", option}); };
-  EXPECT_THAT(train("--exp-name"), HasSubstr("unknown option --exp-name; did you mean --out?"));
-  EXPECT_THAT(train("--checkpoint"), HasSubstr("--resume goes on with a run, and --from starts"));
-  EXPECT_THAT(train("--wandb"), HasSubstr("every run writes TensorBoard's events and metrics.csv"));
-  EXPECT_THAT(Complaint({"eval", "--model", "x"}), HasSubstr("did you mean --policy?"));
-  EXPECT_THAT(Complaint({"fdm", "trim", "--speed", "500"}), HasSubstr("mean --speed-fps?"));
-}
-
-TEST(Usage, SettingsThatAreWrittenOtherwiseAreNamed) {
-  EXPECT_THAT(Complaint({"train", "heading", "--set", "ppo.gamma", "0.9"}),
-              HasSubstr("unexpected argument 0.9; did you mean --set ppo.gamma=0.9?"));
-  EXPECT_THAT(Complaint({"train", "heading", "ppo.lr=3e-4"}),
-              HasSubstr("unexpected argument ppo.lr=3e-4; did you mean --set ppo.learning_rate="));
-  EXPECT_THAT(Complaint({"train", "task=heading", "x=1"}),
-              HasSubstr("unexpected argument x=1 (see skein train --help)"));
-}
-
-TEST(Usage, AnOptionIsNoValueOfAnother) {
-  EXPECT_THAT(Complaint({"train", "heading", "--preset", "--threads", "1"}),
-              HasSubstr("error: --preset needs a value (see skein train --help)"));
-}
-
 TEST(Usage, ExamplesAreOfTheProgramOrOfTheCommandAskedFor) {
   EXPECT_THAT(CallSkein({"--help"}).output, HasSubstr("skein train heading   "));
   EXPECT_THAT(CallSkein({"fdm", "--help"}).output, Not(HasSubstr("skein train heading")));
-}
-
-TEST(Usage, UnknownTasksAndPresetsListTheKnownOnes) {
-  EXPECT_THAT(CallSkein({"train", "heding"}).error,
-              HasSubstr("unknown task heding; did you mean heading?"));
-  const auto preset = [](const char* name) {
-    return Complaint({"train", "heading", "--preset", name});
-  };
-  EXPECT_THAT(preset("fast"), HasSubstr("unknown preset fast of task heading; known presets: "
-                                        "aerosonde, cessna172, default, easy"));
-  EXPECT_THAT(preset("planner"), HasSubstr("; it is one of tracking; known presets: "));
-  EXPECT_THAT(preset("./my.toml"), HasSubstr("; a file of settings is given by --config; "));
 }
 
 TEST(Usage, HelpKeysListsEveryKeyWithItsValue) {
