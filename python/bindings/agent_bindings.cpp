@@ -16,6 +16,7 @@
 #include "envs/task_registry.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/flying_agent.h"
+#include "python/bindings/interpreter_lock.h"
 #include "src/agents/agent_names.h"
 #include "src/agents/policy_file.h"
 #include "src/config/aircraft_choice.h"
@@ -110,7 +111,7 @@ nb::tuple Act(const FlyingAgent& flying, const Rows<const float>& observation,
   std::vector<float> after(state.data(), state.data() + state.size());
   std::vector<float> action(count * static_cast<std::size_t>(flying.action_size));
   {
-    const nb::gil_scoped_release released;
+    const InterpreterUnlocked unlocked;
     flying.agent.Act({seed, 0, policy_step}, static_cast<int>(count), observation.data(),
                      after.data(), action.data());
   }

@@ -22,6 +22,7 @@
 #include "envs/vec_env.h"
 #include "python/bindings/bindings.h"
 #include "python/bindings/flying_agent.h"
+#include "python/bindings/interpreter_lock.h"
 #include "python/bindings/last_states.h"
 #include "python/bindings/settings_text.h"
 #include "python/bindings/shown_state.h"
@@ -70,7 +71,7 @@ class Turn {
  public:
   explicit Turn(std::mutex& mutex) : lock_(mutex, std::try_to_lock) {
     if (lock_.owns_lock()) return;
-    const nb::gil_scoped_release released;
+    const InterpreterUnlocked unlocked;
     lock_.lock();
   }
 
@@ -108,7 +109,7 @@ class BatchEnv {
     const Turn turn(mutex_);
     std::unique_ptr<VecEnv> fresh;
     {
-      const nb::gil_scoped_release released;
+      const InterpreterUnlocked unlocked;
       fresh = Make(env_->num_aircraft(), seed);
     }
     env_ = std::move(fresh);
@@ -126,7 +127,7 @@ class BatchEnv {
   void Observe(const Rows<float>& observation) {
     const Turn turn(mutex_);
     CheckObservation(observation);
-    const nb::gil_scoped_release released;
+    const InterpreterUnlocked unlocked;
     pool_.ForEach(env_->num_tiles(), [&](int tile, int) {
       env_->Observe(tile, observation.data() + FirstOf(tile) * observation_size());
     });
@@ -142,7 +143,7 @@ class BatchEnv {
     Require(reward.shape(0) == rows() && termination.shape(0) == rows() &&
                 terminated.shape(0) == rows() && truncated.shape(0) == rows(),
             "step: one reward, termination and flag for every environment");
-    const nb::gil_scoped_release released;
+    const InterpreterUnlocked unlocked;
     if (last_states_) last_states_->Begin();
     pool_.ForEach(env_->num_tiles(), [&](int tile, int) {
       const std::size_t first = FirstOf(tile);

@@ -14,6 +14,7 @@
 #include "envs/reference/plant.h"
 #include "envs/state/state.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/interpreter_lock.h"
 #include "src/config/usage_error.h"
 #include "src/fdm/fdm_plant.h"
 #include "src/fdm/flight_grid.h"
@@ -84,7 +85,7 @@ std::string TrimGridOf(const Plant& plant, const Row<const double>& altitude_ft,
     return std::vector<double>(row.data(), row.data() + row.size());
   };
   const FlightGrid grid{manoeuvre, numbers(altitude_ft), numbers(true_airspeed_fps)};
-  const nb::gil_scoped_release released;
+  const InterpreterUnlocked unlocked;
   const FlownGrid flown(plant, grid);
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
   for (const GridPoint& point : flown.points()) points.push_back(ToJson(point));
@@ -93,7 +94,7 @@ std::string TrimGridOf(const Plant& plant, const Row<const double>& altitude_ft,
 
 std::string LinearModelsOf(const Plant& plant, const SteadyFlightRequest& request,
                            bool flap_is_scheduled) {
-  const nb::gil_scoped_release released;
+  const InterpreterUnlocked unlocked;
   return ToJson(
              LineariseSteadyFlight(plant, request,
                                    flap_is_scheduled ? FlapMotion::kScheduled : FlapMotion::kFixed))
@@ -102,7 +103,7 @@ std::string LinearModelsOf(const Plant& plant, const SteadyFlightRequest& reques
 
 std::string FlyingQualitiesOf(const Plant& plant, const SteadyFlightRequest& request,
                               const std::string& airplane_class, const std::string& category) {
-  const nb::gil_scoped_release released;
+  const InterpreterUnlocked unlocked;
   return ToJson(AssessSteadyFlight(plant, request, LimitsNamed(airplane_class, category))).dump();
 }
 
@@ -125,7 +126,7 @@ nb::object Simulate(const Plant& plant, const Row<const double>& initial_state,
   RigidBodyState state = StateIn(initial_state);
   std::vector<double> states(state.data(), state.data() + kNumRigidBody);
   {
-    const nb::gil_scoped_release released;
+    const InterpreterUnlocked unlocked;
     for (std::size_t k = 0; k < steps; ++k) {
       state = plant.StepRk4(state, ToControls(controls.data() + k * kNumControls), dt);
       if (!state.allFinite()) {

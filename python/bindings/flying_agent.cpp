@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/interpreter_lock.h"
 
 namespace nb = nanobind;
 
@@ -47,7 +48,7 @@ class PythonPolicy final : public Policy {
   PythonPolicy(const PythonPolicy&) = delete;
   PythonPolicy& operator=(const PythonPolicy&) = delete;
   ~PythonPolicy() override {
-    const nb::gil_scoped_acquire acquired;
+    const InterpreterLocked locked;
     callable_.reset();
   }
 
@@ -57,7 +58,7 @@ class PythonPolicy final : public Policy {
   int action_repeat() const override { return options_.action_repeat; }
 
   void Act(int count, const float* observation, float* state, float* action) const override {
-    const nb::gil_scoped_acquire acquired;
+    const InterpreterLocked locked;
     const nb::object seen = CopyToNumpy(observation, count, options_.observation_size);
     if (options_.state_size == 0) {
       CopyFromPython(callable_(seen), "actions", count, options_.action_size, action);

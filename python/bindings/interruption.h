@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/worker_pool.h"
+#include "python/bindings/interpreter_lock.h"
 #include "src/run/run_signals.h"
 
 namespace skein {
@@ -33,7 +34,7 @@ auto Unlocked(WorkerPool& pool, SaveSignal save, const Work& work) {
   auto result = [&] {
     const RunSignals signals(pool, save);
     HandleSignals();  // that came before
-    const nanobind::gil_scoped_release released;
+    const InterpreterUnlocked unlocked;
     auto done = work();
     stop_signal = signals.StopSignal();
     return done;

@@ -10,6 +10,7 @@
 #include "envs/step_memory.h"
 #include "envs/vec_env.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/interpreter_lock.h"
 #include "src/bench/machine.h"
 #include "src/config/program_config.h"
 
@@ -22,7 +23,7 @@ namespace {
 /// actions: what the environment is measured against.
 double VecEnvSeconds(const ProgramConfig& config, const Rows<const float>& action, int threads,
                      int steps) {
-  const nb::gil_scoped_release released;
+  const InterpreterUnlocked unlocked;
   const std::size_t count = action.shape(0);
   WorkerPool pool(threads);
   VecEnv env(config.train.env, static_cast<int>(count), 0);

@@ -56,6 +56,8 @@ void BindNames(nb::module_& module) {
 }  // namespace skein
 
 NB_MODULE(_skein, module) {
+  // What a daemon thread still has when the interpreter goes away is no leak.
+  nanobind::set_leak_warnings(false);
   module.doc() = "Skein's extension module; its API is that of the package skein.";
   skein::BindErrors(module);
   skein::BindNames(module);

@@ -9,6 +9,7 @@
 
 #include "base/worker_pool.h"
 #include "python/bindings/bindings.h"
+#include "python/bindings/interpreter_lock.h"
 #include "python/bindings/interruption.h"
 #include "src/agents/low_level_option.h"
 #include "src/agents/policy_file.h"
@@ -51,7 +52,7 @@ void TrainUnlocked(const nb::object& callback, bool progress, WorkerPool& pool, 
   watch.prints = progress;
   if (!callback.is_none()) {
     watch.goes_on = [&](const IterationReport& report) {
-      const nb::gil_scoped_acquire acquired;
+      const InterpreterLocked locked;
       try {
         return !callback(ToDict(report)).is(nb::bool_(false));
       } catch (...) {

@@ -12,7 +12,17 @@ from numpy.typing import NDArray
 
 from skein import _skein
 from skein._skein import Config, ConfigurationError
-from skein.checks import MOST_ENVIRONMENTS, MOST_POLICY_STEP, MOST_SEED, MOST_SIZE, is_vector, rows, text, whole_number
+from skein.checks import (
+    MOST_ENVIRONMENTS,
+    MOST_POLICY_STEP,
+    MOST_SEED,
+    MOST_SIZE,
+    is_vector,
+    rows,
+    text,
+    truth_value,
+    whole_number,
+)
 from skein.configuration import Task, configure
 from skein.messages import in_words_of_python
 
@@ -170,7 +180,7 @@ def load_policy(path: str | os.PathLike[str], *, sampled: bool = False, seed: in
     if not (file := text("path", path)):
         raise ConfigurationError("path must name a policy file, checkpoint or run, and is empty")
     with in_words_of_python():
-        core = _skein.load_agent(file, bool(sampled))
+        core = _skein.load_agent(file, truth_value("sampled", sampled))
     return Agent._of(core, seed, partial(load_policy, path, sampled=sampled, seed=seed))
 
 

@@ -54,6 +54,13 @@ def whole_number(name: str, value: Any, least: int, most: int) -> int:
     raise ConfigurationError(f"{name} must be a whole number from {least} to {most}, not {shown(value)}")
 
 
+def truth_value(name: str, value: Any) -> bool:
+    """True or False, NumPy's too."""
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    raise ConfigurationError(f"{name} must be True or False, not {shown(value)}")
+
+
 def number(name: str, value: Any) -> float:
     """A finite number."""
     try:

@@ -61,9 +61,14 @@ _DERIVED: dict[str, Callable[[FlightColumns], Any]] = {
 }
 
 
+def _read_only(column: NDArray[Any]) -> NDArray[Any]:
+    column.flags.writeable = False
+    return column
+
+
 class FlightColumns(Mapping[str, NDArray[Any]]):
     """What a function that rewards or terminates is given: columns by name, one number for each aircraft, float32
-    (num_envs,), in the unit of its name.
+    (num_envs,), in the unit of its name. They are read-only: reward and terminated see the same.
 
     The state at the end of the policy step, or at the end of the episode if that came before:
       those of FlightVectorEnv.state(): u_fps, v_fps, w_fps (body axes, over ground), p_rad_s, q_rad_s, r_rad_s,
@@ -83,13 +88,13 @@ class FlightColumns(Mapping[str, NDArray[Any]]):
     """
 
     def __init__(self, columns: dict[str, NDArray[Any]]) -> None:
-        self._columns = columns
+        self._columns = {name: _read_only(column) for name, column in columns.items()}
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name not in self._columns:
             if name not in _DERIVED:
                 raise UnknownName(f'there is no column "{name}"; known: {", ".join(self)}')
-            self._columns[name] = _DERIVED[name](self)
+            self._columns[name] = _read_only(_DERIVED[name](self))
         return self._columns[name]
 
     def __contains__(self, name: object) -> bool:

@@ -38,6 +38,7 @@ from skein.checks import (
     rows,
     shown,
     text,
+    truth_value,
     whole_number,
 )
 from skein.configuration import Task, configure
@@ -247,7 +248,7 @@ class FlightVectorEnv(_Flight, VectorEnv[FloatArray, FloatArray, NDArray[Any]]):
     ) -> None:
         _require_no_rendering(render_mode)
         configured = configure(task, **config)
-        flown = configured.evaluation() if evaluation else configured
+        flown = configured.evaluation() if truth_value("evaluation", evaluation) else configured
         self._begin_flight(flown, num_envs, threads, low_level, agent, reward, terminated)
         self.num_envs = int(num_envs)  # an integer of NumPy may be too narrow to count steps with
         self.single_observation_space = _observation_space(self._core)
@@ -367,7 +368,7 @@ class FlightEnv(_Flight, gymnasium.Env[FloatArray, FloatArray]):
         configured = configure(task, **config)
         if _staggers_by_preset(task, config):  # which serves batches: here it would only cut the first episode
             configured = configure(configured, env={"stagger_clocks": False})
-        flown = configured.evaluation() if evaluation else configured
+        flown = configured.evaluation() if truth_value("evaluation", evaluation) else configured
         self._begin_flight(flown, 1, 1, low_level, agent, reward, terminated)
         self.observation_space = _observation_space(self._core)
         self.action_space = _action_space(self._core)

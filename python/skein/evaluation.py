@@ -18,6 +18,7 @@ from skein.agents import Agent, AgentLike, agent_of
 from skein.checks import MOST_EPISODES, MOST_SEED, MOST_THREADS, shown, text, whole_number
 from skein.configuration import Task, configure
 from skein.messages import in_words_of_python
+from skein.training import Run
 
 if TYPE_CHECKING:
     import pandas
@@ -170,6 +171,8 @@ def _task_of(what: str, agent: AgentLike, task: Task, config: Mapping[str, Any])
     if not task and isinstance(agent, (str, os.PathLike)) and _is_policy_or_run(agent):
         path = shown(os.fspath(agent))
         raise ConfigurationError(f"{what}: {path} is a path and no agent: skein.load_policy makes one")
+    if not task and isinstance(agent, Run):
+        raise ConfigurationError(f"{what}: a run is no agent: its policy is")
     if not task:
         raise ConfigurationError(f"{what}: task is needed: the agent does not say its own")
     return task

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any, Union
 
 import numpy as np
@@ -50,7 +50,7 @@ class _Plant:
 class Trim:
     """Steady flight, and the controls that keep it: skein.trim finds it.
 
-    `state` is float64 (13,) in the order of skein.STATE_NAMES: u, v, w (body axes, ft/s), p, q, r (rad/s), north, east,
+    `state` and `controls` are read-only; copies are not. `state` is float64 (13,) in the order of skein.STATE_NAMES: u, v, w (body axes, ft/s), p, q, r (rad/s), north, east,
     down (ft), and the attitude's quaternion q0, qx, qy, qz. `controls` is float64 (5,) in the order of
     skein.CONTROL_NAMES: thrust (lbf), elevator, aileron, rudder and leading-edge flap (deg).
 
@@ -91,6 +91,14 @@ class Trim:
     _plant: _Plant = field(repr=False)
     _request: _Request = field(repr=False)
 
+    def __post_init__(self) -> None:
+        # Changed in place, they would be of another flight than the figures, and than linear_models.
+        self.state.flags.writeable = self.controls.flags.writeable = False
+
+    def __setstate__(self, pickled: dict[str, Any]) -> None:
+        self.__dict__.update(pickled)
+        self.__post_init__()
+
 
 @dataclass(frozen=True, eq=False)
 class TrimGrid:
@@ -121,7 +129,7 @@ class TrimGrid:
         """float64 (n, m): a figure of every point, not a number where there is no trim: those of skein.Trim that are
         single numbers, such as "excess_power_fps" and "throttle", with their units; "altitude_ft", "speed_fps"."""
         found = [[point.get(name, np.nan) for point in row] for row in self.points]
-        known = {key for row in self.points for point in row for key, value in point.items() if _is_number(value)}
+        known = {"altitude_ft", "speed_fps", *(figure.name for figure in fields(Trim) if figure.type == "float")}
         if name not in known:
             raise UnknownName(f"{shown(name)}: no figure; there are {', '.join(sorted(known))}")
         return np.array(found, np.float64)
@@ -441,10 +449,6 @@ def _grid_axis(name: str, values: Any, above: float) -> DoubleArray:
     if axis.size == 0 or not np.isfinite(axis).all() or not (axis > above).all():
         raise ConfigurationError(f"{name} must hold finite numbers" + (" above 0" if above == 0 else ""))
     return axis
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def _require_trim(what: str, point: Any) -> None:

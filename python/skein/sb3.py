@@ -36,7 +36,8 @@ class VecEnv(vec_env.VecEnv):
 
     def reset(self) -> vec_env.base_vec_env.VecEnvObs:
         """Begins episodes: those of the seed if seed() was called, else the next ones."""
-        observation, _ = self.envs.reset(seed=self._seeds[0])
+        options = next((asked for asked in self._options if asked), None)
+        observation, _ = self.envs.reset(seed=self._seeds[0], options=options)
         self._reset_seeds()
         self._reset_options()
         return observation

@@ -13,7 +13,7 @@ import numpy as np
 from skein import _skein
 from skein._skein import Config, ConfigurationError, Error
 from skein.agents import Agent, load_policy
-from skein.checks import MOST_THREADS, reason_of, text, whole_number
+from skein.checks import MOST_THREADS, reason_of, text, truth_value, whole_number
 from skein.configuration import Task, configure
 from skein.messages import in_words_of_python
 
@@ -31,7 +31,8 @@ class Run:
         Raises:
             Error: the directory holds no run.
         """
-        self.path = pathlib.Path(text("path", path))
+        # A later change of the working directory does not lose it.
+        self.path = pathlib.Path(text("path", path)).absolute()
         if not (self.path / "config.toml").is_file():
             raise Error(f"{self.path}: not the directory of a run (there is no config.toml in it)")
 
@@ -85,7 +86,7 @@ class Run:
         asked = _asked(callback)
         whole_number("threads", threads, 0, MOST_THREADS)
         with in_words_of_python():
-            _skein.resume(str(self.path), threads, bool(progress), asked)
+            _skein.resume(str(self.path), threads, truth_value("progress", progress), asked)
         return self
 
     def _table(self, name: str) -> pandas.DataFrame:
@@ -122,8 +123,9 @@ def train(
     Args:
         task, config: what is trained and how (skein.configure).
         out: directory of the run, which must not hold one already.
-        callback: is given every iteration's figures (those of metrics.csv); False ends the run, saved, so that
-            Run.resume goes on. What it raises does the same, and comes through.
+        callback: is given every iteration's figures (those of metrics.csv; None where a cell there would be empty,
+            such as the success rate before an episode has ended); False ends the run, saved, so that Run.resume goes
+            on. What it raises does the same, and comes through.
         start_from: a run or policy whose networks it starts from.
         low_level: as of skein.make_vec.
         threads: 0: one for each CPU it may use. Results do not depend on it.
@@ -141,7 +143,7 @@ def train(
         raise ConfigurationError("out must name the directory of the run, and is empty")
     start, below = text("start_from", start_from), text("low_level", low_level)
     with in_words_of_python():
-        _skein.train(configured, directory, start, below, threads, bool(progress), asked)
+        _skein.train(configured, directory, start, below, threads, truth_value("progress", progress), asked)
     return Run(out)
 
 

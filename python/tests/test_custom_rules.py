@@ -97,6 +97,17 @@ def test_targets_and_errors_of_a_task_file_are_its_own_in_their_order():
     assert "Those of a task file are in its order; of errors that it has not, zeros." in skein.FlightColumns.__doc__
 
 
+def test_one_function_does_not_change_what_the_other_sees():
+    def changed(at):
+        at["altitude_ft"][:] = 0
+
+    for rules in ({"reward": changed}, {"terminated": changed}):
+        envs = skein.make_vec("heading", 4, **rules)
+        envs.reset(seed=1)
+        with pytest.raises(ValueError, match="read-only"):
+            envs.step(np.zeros((4, 4)))
+
+
 def test_columns_are_a_mapping():
     def reward(at):
         assert "altitude_ft" in at and "altitude_m" not in at and at.get("altitude_m") is None

@@ -167,6 +167,23 @@ def test_gravity_and_drag_rise_are_the_aircrafts_world():
         skein.trim(3000, 80, aircraft="aerosonde", drag_rise=True)
 
 
+def test_a_grid_without_a_flight_has_the_figures_of_one_with_flights():
+    none, flown = skein.trim_grid([15000], [50]), skein.trim_grid([15000], [500])
+    figures = {name for name, value in flown.points[0][0].items() if type(value) in (int, float)}
+    for name in sorted(figures - {"altitude_ft", "speed_fps"}):
+        assert np.isnan(none[name]).all() and np.isfinite(flown[name]).all()
+    with pytest.raises(skein.ConfigurationError, match=", ".join(sorted(figures))):
+        none["speed"]
+
+
+def test_the_arrays_of_a_trim_stay_those_of_the_flight():
+    trim = skein.trim(15000, 500)
+    for array in (trim.state, trim.controls, pickle.loads(pickle.dumps(trim)).controls):
+        with pytest.raises(ValueError, match="read-only"):
+            array[1] += 5
+    trim.controls.copy()[1] += 5
+
+
 def test_a_grid_has_the_points_trimmed_alone():
     grid = skein.trim_grid([5000, 15000], np.array([100.0, 500, 700]))
     assert grid.flown.tolist() == [[False, True, True]] * 2

@@ -61,6 +61,76 @@ def test_ctrl_c_is_a_keyboard_interrupt(call, delay, tmp_path):
     assert float(times[1][0]) - float(times[0][0]) < MOST_SECONDS
 
 
+TWICE = """
+import os, signal, threading, time
+import numpy as np
+import skein
+signal.signal(signal.SIGINT, signal.default_int_handler)
+def interrupt():
+    for _ in range(2):
+        time.sleep(1)
+        os.kill(os.getpid(), signal.SIGINT)
+def slow(given):
+    time.sleep(100)
+    return np.zeros((len(given), 4), np.float32)
+threading.Thread(target=interrupt).start()
+try:
+    {call}
+except KeyboardInterrupt:
+    print("interrupted")
+finally:
+    print("cleared up")
+"""
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        'skein.train("heading", "run", callback=slow, progress=False)',
+        'skein.evaluate(slow, "heading", episodes=2, threads=1)',
+    ],
+)
+def test_a_second_ctrl_c_interrupts_what_python_runs(call, tmp_path):
+    settings = 'preset="quick", **{"run.total_steps": 10**6}' if "train" in call else ""
+    command = [sys.executable, "-c", TWICE.format(call=call.replace(")", f", {settings})") if settings else call)]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, timeout=90)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "interrupted\ncleared up\n"
+
+
+AT_EXIT = """
+import threading, time
+import numpy as np
+import skein
+env = skein.make("heading")
+env.reset(seed=1)
+envs = skein.make_vec("heading", 64)
+envs.reset(seed=1)
+still = np.zeros((64, 4), np.float32)
+def zeros(seen):
+    return np.zeros((len(seen), 4), np.float32)
+def work():
+    while True:
+        {call}
+threading.Thread(target=work, daemon=True).start()
+time.sleep(0.5)
+"""
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "env.step([0, 0, 0, 0])[2] and env.reset()",
+        "envs.step(still)",
+        "skein.trim_grid([15000], [500])",
+        'skein.evaluate(zeros, "heading", episodes=1, threads=1)',
+    ],
+)
+def test_a_daemon_thread_does_not_disturb_the_end_of_the_program(call):
+    done = subprocess.run([sys.executable, "-c", AT_EXIT.format(call=call)], capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 TINY = {
     "network.hidden_size": 16, "network.gru_size": 16, "ppo.num_aircraft": 64, "ppo.rollout_steps": 16,
     "ppo.chunk_length": 8, "ppo.minibatches": 2, "run.total_steps": 6 * 64 * 16 * 5, "evaluation.final_episodes": 8,

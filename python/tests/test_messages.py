@@ -93,3 +93,23 @@ def test_levels_of_conditions_may_be_numbers_by_their_types_too():
     for function in (skein.configure, skein.make, skein.make_vec):
         annotation = inspect.signature(function).parameters["conditions"].annotation
         assert annotation == "Sequence[str] | Mapping[str, str | float]"
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: skein.make("heading", evaluation="no"),
+        lambda: skein.make_vec("heading", 4, evaluation=1),
+        lambda: skein.train("heading", "unused", progress="no"),
+        lambda: skein.load_policy(ROOT / "policies" / "heading.skein", sampled="no"),
+    ],
+)
+def test_a_truth_value_is_one(call):
+    with pytest.raises(skein.ConfigurationError, match="(evaluation|progress|sampled) must be True or False, not "):
+        call()
+
+
+def test_a_run_is_told_from_its_policy(tmp_path):
+    (tmp_path / "config.toml").write_text("")
+    with pytest.raises(skein.ConfigurationError, match="evaluate: a run is no agent: its policy is"):
+        skein.evaluate(skein.Run(tmp_path))

@@ -3,8 +3,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <iterator>
 
 #include "base/error.h"
 #include "train/files/file_descriptor.h"
@@ -16,14 +18,20 @@ namespace {
 std::atomic<WorkerPool*> stopped_pool{nullptr};
 std::atomic<int> stop_signal{0};
 std::atomic<bool> save_requested{false};
+using Handler = void (*)(int);
+/// What handled each of kStopSignals before.
+std::atomic<Handler> outer_handlers[3];
+constexpr int kStopSignals[] = {SIGINT, SIGTERM, SIGHUP};
 static_assert(std::atomic<WorkerPool*>::is_always_lock_free &&
-              std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+              std::atomic<Handler>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
+              std::atomic<bool>::is_always_lock_free);
 
 void OnStop(int signal) {
   int none = 0;
   if (!stop_signal.compare_exchange_strong(none, signal)) {
-    // Once handled is enough: the next one acts as if no handler were there.
-    std::signal(signal, SIG_DFL);
+    // Once handled is enough: the next one acts as if this handler were not there.
+    const auto* const known = std::find(std::begin(kStopSignals), std::end(kStopSignals), signal);
+    std::signal(signal, outer_handlers[known - std::begin(kStopSignals)]);
     std::raise(signal);
     return;
   }
@@ -49,9 +57,13 @@ RunSignals::RunSignals(WorkerPool& pool, SaveSignal save) : pool_(pool), handles
   outer_pool_ = stopped_pool.exchange(&pool);
   outer_signal_ = stop_signal.exchange(0);
   save_requested = false;
-  Install(SIGINT, OnStop);
-  Install(SIGTERM, OnStop);
-  if (!IgnoresHangUp()) Install(SIGHUP, OnStop);
+  for (std::size_t i = 0; i < std::size(kStopSignals); ++i) {
+    const int signal = kStopSignals[i];
+    if (signal == SIGHUP && IgnoresHangUp()) continue;
+    const Handler outer = Install(signal, OnStop);
+    // Of several objects the outermost one's.
+    if (outer != OnStop) outer_handlers[i] = outer;
+  }
   if (save == SaveSignal::kTaken) Install(SIGUSR1, OnSave);
   Install(SIGPIPE, SIG_IGN);
 }
@@ -65,7 +77,7 @@ RunSignals::~RunSignals() {
   stop_signal = outer_signal_;
 }
 
-void RunSignals::Install(int signal, void (*handler)(int)) {
+RunSignals::Handler RunSignals::Install(int signal, Handler handler) {
   struct sigaction action {};
   action.sa_handler = handler;
   sigemptyset(&action.sa_mask);
@@ -75,6 +87,7 @@ void RunSignals::Install(int signal, void (*handler)(int)) {
     throw Error("cannot handle signals: " + SystemReason());
   }
   replaced_.push_back({signal, before});
+  return before.sa_handler;
 }
 
 int RunSignals::StopSignal() const {

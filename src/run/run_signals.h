@@ -12,11 +12,12 @@ namespace skein {
 enum class SaveSignal { kTaken, kLeft };
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP ask a pool to stop and SIGUSR1 asks for a save
-/// instead of ending the process. A second one that asks to stop ends it at once, as by default. A
-/// SIGHUP that was ignored (nohup) stays so. SIGPIPE is ignored: a reader of the progress that goes
-/// away is no reason to stop. What handled the signals before (an outer one of these, or Python)
-/// handles them again after it. On threads beside the process's main one it does nothing: the
-/// signals are that one's.
+/// instead of ending the process. A second one that asks to stop does what it did before the object
+/// was there: by default it ends the process at once, and in Python it interrupts what Python runs.
+/// A SIGHUP that was ignored (nohup) stays so. SIGPIPE is ignored: a reader of the progress that
+/// goes away is no reason to stop. What handled the signals before (an outer one of these, or
+/// Python) handles them again after it. On threads beside the process's main one it does nothing:
+/// the signals are that one's.
 class RunSignals {
  public:
   /// Throws Error if the system refuses a handler.
@@ -38,7 +39,9 @@ class RunSignals {
     int signal;
     struct sigaction handler;
   };
-  void Install(int signal, void (*handler)(int));
+  using Handler = void (*)(int);
+  /// Returns what handled the signal before.
+  Handler Install(int signal, Handler handler);
 
   WorkerPool& pool_;
   bool handles_;
