@@ -23,7 +23,7 @@ CpuFacts ReadCpuFacts(std::istream& cpuinfo);
 /// "SIMD target avx512, 2 threads": what the pool's workers compute with.
 std::string DescribeWorkers(const WorkerPool& pool);
 
-/// "version 0.2.0 of commit ... by GNU 12.2.0, SIMD target avx512": what bits depend on beside the
+/// "version 0.3.0 of commit ... by GNU 12.2.0, SIMD target avx512": what bits depend on beside the
 /// configuration.
 std::string DescribeProgram();
 

@@ -5,7 +5,7 @@ namespace skein {
 
 /// What this program was built from and how.
 struct BuildInfo {
-  const char* version;  ///< "0.2.0"
+  const char* version;  ///< "0.3.0"
   /// Of the source tree; behind it "-dirty" if changed, and then a hash of what changed, if builds
   /// read it; or "unknown".
   const char* commit;
