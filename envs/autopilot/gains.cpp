@@ -53,9 +53,7 @@ AutopilotVariant AutopilotOf(const std::string& name) {
     if (name == autopilot.name) return autopilot.variant;
   }
   std::string known;
-  for (const Registration& autopilot : kAutopilots) {
-    known += (known.empty() ? "" : ", ") + std::string(autopilot.name);
-  }
+  for (const std::string& other : AutopilotNames()) known += (known.empty() ? "" : ", ") + other;
   throw Error("unknown autopilot \"" + name + "\"" + DidYouMean(name, AutopilotNames()) +
               "; known: " + known);
 }

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -60,14 +59,9 @@ void WriteRecords(const FlightOptions& flight, const std::string& manner,
   if (!flight.acmi.empty()) WriteFlightsAcmi(flight, flight.acmi, {flown});
 }
 
-bool IsThere(const std::string& path) {
-  std::error_code failure;
-  return std::filesystem::exists(path, failure);
-}
-
 /// Throws UsageError on a policy that is called as an agent of `skein compare`, or nearly as one.
 void RefuseNearAgentNames(const std::string& policy) {
-  if (policy == kUntrained || IsThere(policy)) return;
+  if (IsPolicyThere(policy)) return;
   if (const std::string file = PolicyFileOfAgent(policy); !file.empty()) {
     throw UsageError(fmt::format("--policy {}: it takes the file or run alone: {}", policy, file));
   }

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iterator>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -73,11 +72,6 @@ constexpr CommandElsewhere kCommands[] = {{"evaluate play enjoy test", "eval"},
 
 constexpr std::pair<const char*, const char*> kUnits[] = {
     {"-ft-s2", "ft/s2"}, {"-deg-s", "deg/s"}, {"-fps", "ft/s"}, {"-ft", "ft"}, {"-deg", "deg"}};
-
-bool IsAmong(const std::string& name, const char* names) {
-  std::istringstream words(names);
-  return std::count(std::istream_iterator<std::string>(words), {}, name) > 0;
-}
 
 }  // namespace
 

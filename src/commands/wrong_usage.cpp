@@ -181,20 +181,21 @@ std::string OtherwiseWritten(const CLI::App& command, const std::string& option)
   return "";
 }
 
-/// The option whose name is near, the dashes apart.
+std::string WithoutDashes(const std::string& option) {
+  return option.substr(std::min(option.find_first_not_of('-'), option.size()));
+}
+
+/// "; did you mean --steps?" for --stpes; dashes are no letters that agree. Empty if none is near.
 std::string NearestOption(const CLI::App& command, const std::string& option) {
-  const std::size_t begin = option.find_first_not_of('-');
-  if (begin == std::string::npos) return "";
   std::vector<std::string> names;
-  for (const std::string& own : OptionNames(command)) names.push_back(own.substr(2));
-  const std::string nearest = NearestName(option.substr(begin), names);
+  for (const std::string& own : OptionNames(command)) names.push_back(WithoutDashes(own));
+  const std::string nearest = NearestName(WithoutDashes(option), names);
   return nearest.empty() ? "" : DidYouMeanOption(option, "--" + nearest);
 }
 
 /// Whether the command takes `option`, "--task", as an argument without a name.
 bool TakesWithoutName(const CLI::App& command, const std::string& option) {
-  const std::size_t begin = std::min(option.find_first_not_of('-'), option.size());
-  const CLI::Option* const argument = command.get_option_no_throw(option.substr(begin));
+  const CLI::Option* const argument = command.get_option_no_throw(WithoutDashes(option));
   return argument != nullptr && argument->get_positional();
 }
 
@@ -289,7 +290,7 @@ std::string WrongUsage(const CLI::App& program, const CLI::ParseError& error) {
   // What stands before the command is left with the program, which has hardly an option itself.
   for (const std::string& argument : program.remaining()) {
     if (&deepest == &program || argument.rfind('-', 0) != 0) continue;
-    const std::string name = argument.substr(0, argument.find('='));
+    const std::string name = SplitAssignment(argument).first;
     const std::string wrong = HasOption(deepest, name) ? name + " is written behind the command"
                                                        : UnknownOption(deepest, argument);
     return fmt::format("{} (see {} --help)", wrong, CommandPath(program));

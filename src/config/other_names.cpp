@@ -81,6 +81,11 @@ std::vector<SettingOfOthers> SettingsOfOthers() {
   return {std::begin(kSettings), std::end(kSettings)};
 }
 
+bool IsAmong(const std::string& name, const char* names) {
+  std::istringstream words(names);
+  return std::count(std::istream_iterator<std::string>(words), {}, name) > 0;
+}
+
 std::string WrittenAsKey(const std::string& name) {
   std::string written = name.substr(std::min(name.find_first_not_of('-'), name.size()));
   for (char& c : written) {
@@ -93,10 +98,8 @@ const SettingOfOthers* FindSettingOfOthers(const std::string& name) {
   const std::string written = WrittenAsKey(name);
   const std::string last_part = written.substr(written.rfind('.') + 1);
   const auto* const found = std::find_if(
-      std::begin(kSettings), std::end(kSettings), [&last_part](const SettingOfOthers& setting) {
-        std::istringstream names(setting.names);
-        return std::count(std::istream_iterator<std::string>(names), {}, last_part) > 0;
-      });
+      std::begin(kSettings), std::end(kSettings),
+      [&last_part](const SettingOfOthers& setting) { return IsAmong(last_part, setting.names); });
   return found == std::end(kSettings) ? nullptr : found;
 }
 

@@ -17,6 +17,9 @@ struct SettingOfOthers {
 /// so of NeuralPlane and LAG), Gymnasium and Isaac Lab.
 std::vector<SettingOfOthers> SettingsOfOthers();
 
+/// Whether `name` is one of `names`, between which there are blanks.
+bool IsAmong(const std::string& name, const char* names);
+
 /// A key's or an option's name as keys are written: "--Num-Envs" is "num_envs".
 std::string WrittenAsKey(const std::string& name);
 
